@@ -103,7 +103,7 @@ std::string CircleSearch::text(const Objects& circle) {
   const bool devices = std::ranges::all_of(
       circle, [](const TechnologyObject* one) { return one->kind == ObjectKind::MCO_305; });
   return (devices ? "devices follow each other in a circle: "
-                  : "a device leads itself by way of what it follows: ") +
+                  : "a device leads itself through what it follows: ") +
          path + "; allowed: leave " + (circle.size() == 2 ? "it" : "one of them") + " out: " + allowed;
 }
 

@@ -275,7 +275,7 @@ Json axis_behind(const Texts& leading) {
 
 TEST(DevicesInAProject, AreRefusedWhereAnAxisThatMayFollowThemLeadsThem) {
   const std::string told =
-      "/technology_objects/Labeller/master/follows: a device leads itself by way of what it follows: "
+      "/technology_objects/Labeller/master/follows: a device leads itself through what it follows: "
       "'Labeller' follows 'Stacker', which may follow 'Labeller'; allowed: leave one of them out: "
       "'follows' of 'Labeller', 'Labeller' among the leading_values of 'Stacker'\n";
   const Json device = device_behind("Stacker"), axis = axis_behind({"Belt", "Labeller"});
@@ -290,7 +290,7 @@ TEST(DevicesInAProject, AreRefusedInALongCircleOfDevicesAndAxesOnce) {
                {"Folder", axis_behind({"Stacker"})},
                {"Filler", device_behind("Labeller")},
                {"Packer", device_behind("Filler", "encoder_output_of")}}),
-      "/technology_objects/Labeller/master/follows: a device leads itself by way of what it follows: "
+      "/technology_objects/Labeller/master/follows: a device leads itself through what it follows: "
       "'Labeller' follows 'Folder', which may follow 'Stacker', which may follow 'Packer', which follows "
       "'Filler', which follows 'Labeller'; allowed: leave one of them out: 'follows' of 'Labeller', "
       "'Stacker' among the leading_values of 'Folder', 'Packer' among the leading_values of "
@@ -312,7 +312,7 @@ TEST(DevicesInAProject, AreRefusedInACircleOverAnEncoderAtAnAxis) {
   EXPECT_EQ(
       told_of(
           {{"Labeller", device_behind("Wheel")}, {"Wheel", wheel}, {"Stacker", axis_behind({"Labeller"})}}),
-      "/technology_objects/Labeller/master/follows: a device leads itself by way of what it follows: "
+      "/technology_objects/Labeller/master/follows: a device leads itself through what it follows: "
       "'Labeller' follows 'Wheel', which sits on 'Stacker', which may follow 'Labeller'; allowed: leave "
       "one of them out: 'follows' of 'Labeller', 'follows' of 'Wheel', 'Labeller' among the "
       "leading_values of 'Stacker'\n");
@@ -328,7 +328,7 @@ TEST(DevicesInAProject, AreRefusedInACircleOverALeadingAxisProxy) {
   const LoadedProject loaded = load_project(json.dump());
   ASSERT_EQ(loaded.problems.size(), 1u);
   EXPECT_EQ(loaded.problems[0].text,
-            "a device leads itself by way of what it follows: 'Labeller' follows 'Line', which has the value "
+            "a device leads itself through what it follows: 'Labeller' follows 'Line', which has the value "
             "of 'Stacker', which may follow 'Labeller'; allowed: leave one of them out: 'follows' of "
             "'Labeller', the transfer area 'line', 'Labeller' among the leading_values of 'Stacker'");
 }
