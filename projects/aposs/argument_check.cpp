@@ -192,7 +192,8 @@ class Check {
     const std::string_view options = mco305::options_of(before().value);
     if (!options.empty()) return std::string(options);
     const mco305::Parameter& of = *numbered(before().value);
-    return std::to_string(of.lowest) + " to " + std::to_string(of.highest) +
+    const bool but_nothing = of.lowest < 0 && !is_value(before().value, 0);
+    return std::to_string(of.lowest) + " to " + std::to_string(of.highest) + (but_nothing ? ", not 0" : "") +
            (of.decimals == 0 ? "" : ", in thousandths");
   }
 

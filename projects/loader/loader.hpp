@@ -93,6 +93,8 @@ struct TransferSections {
 };
 /// When the objects are loaded.
 void load_transfer_areas(const TransferSections& sections, const Loading& loading);
+/// Refuses devices that lead themselves, through whatever they follow. When the transfer areas are loaded.
+void refuse_circles(const JsonValue& objects, const Loading& loading);
 
 void load_modbus(const JsonValue* modbus, const Loading& loading);
 void load_trace(const JsonValue& trace, const Loading& loading);

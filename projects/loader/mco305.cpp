@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "projects/aposs/compiler.hpp"
 #include "projects/aposs/parameter_names.hpp"
@@ -19,7 +20,6 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMaximumDevices = 4096;  // in a chain of followers
 constexpr std::size_t kLargestParameterFile = 1 << 20;
 constexpr int kInputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 18, 19, 27, 29, 32, 33};
 constexpr int kOutputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 21, 22, 27, 29};
@@ -45,10 +45,11 @@ class DeviceLoader {
   void store(std::int32_t number, std::int32_t value, const JsonValue& json);
   void warn_without_effect(std::int32_t number, std::int32_t value, const JsonValue& json) const;
   void load_parameter_file(const JsonValue& json);
+  void warn_of_windows(const JsonValue& json) const;
   void load_drive(const JsonValue& json);
   void load_master(const JsonValue& json);
   void load_counts(const JsonValue& json);
-  void refuse_circle(const JsonValue& json);
+  void load_markers(const JsonValue& json, mco305::MarkerTrackSettings& markers);
   template <std::size_t n>
   std::optional<std::size_t> line(const std::string& name, const JsonValue& json, const int (&allowed)[n]);
   void load_wiring(const Fields& fields);
@@ -167,6 +168,31 @@ void DeviceLoader::load_parameters(const JsonValue& json, bool from_file) {
     if (name != "file" || from_file) load_parameter(name, *value);
 }
 
+/// A window that is wider than the distance of its markers: told where it stands, else where the distance
+/// does.
+void DeviceLoader::warn_of_windows(const JsonValue& json) const {
+  const auto name = [](std::int32_t number) {
+    return aposs::parameter_text(number) + " " +
+           std::string(mco305::parameters()[mco305::parameter_index(number)].mnemonic);
+  };
+  const auto given = [&](std::int32_t number) {
+    const auto found = given_.find(number);
+    return found != given_.end() ? json.find(found->second) : nullptr;
+  };
+  for (const auto& [window, distance] : {std::pair{mco305::kSyncMWinM, mco305::kSyncMPulsM},
+                                         std::pair{mco305::kSyncMWinS, mco305::kSyncMPulsS}}) {
+    const std::int32_t has = device_.parameters()[window], highest = device_.parameters()[distance];
+    if (has <= highest) continue;
+    const JsonValue* at = given(window);
+    if (at == nullptr) at = given(distance);
+    if (at == nullptr) at = json.find("file");
+    problems_.warn(at != nullptr ? *at : json,
+                   name(window) + " = " + std::to_string(has) +
+                       " is wider than the distance of the markers; allowed: 0 to " +
+                       std::to_string(highest) + ", which is " + name(distance));
+  }
+}
+
 void DeviceLoader::load_drive(const JsonValue& json) {
   const std::size_t model = read_variant(json, keys::kDeviceDrives, problems_).value_or(0);
   const Fields fields(json, keys::kDeviceDrives, model, problems_);
@@ -188,6 +214,17 @@ void DeviceLoader::load_counts(const JsonValue& json) {
   if (units) device_.master.units = units->number;
 }
 
+void DeviceLoader::load_markers(const JsonValue& json, mco305::MarkerTrackSettings& markers) {
+  const Fields fields = read_struct(json, keys::kMarkers, markers, loading_);
+  const JsonValue* const noise = fields["noise"];
+  const double highest = 0.5 * markers.period;
+  if (noise != nullptr && highest > 0.0 && markers.noise > highest)
+    problems_.warn(*noise, noise->shown() +
+                               " is more than half the period: markers may change places; allowed without "
+                               "this warning: 0 to " +
+                               decimal_text(highest));
+}
+
 void DeviceLoader::load_master(const JsonValue& json) {
   const Fields fields(json, keys::kDeviceMaster, problems_);
   DeviceMaster& master = device_.master;
@@ -199,28 +236,13 @@ void DeviceLoader::load_master(const JsonValue& json) {
     master.signal = static_cast<const DINT*>(found->address);
   if (const JsonValue* const counts = fields["counts_per_unit"]) load_counts(*counts);
   if (const JsonValue* const markers = fields["markers"])
-    read_struct(*markers, keys::kMarkers, device_.settings.master_marks, loading_);
+    load_markers(*markers, device_.settings.master_marks);
   const int given = (master.follows != nullptr ? 1 : 0) + (master.encoder_output_of != nullptr ? 1 : 0) +
                     (master.signal != nullptr ? 1 : 0);
   if (given > 1)
     problems_.report(json,
                      "a master encoder is turned by several; allowed is one of 'follows', 'signal', "
                      "'encoder_output_of'");
-  refuse_circle(json);
-}
-
-/// The device of a circle that is read last finds it.
-void DeviceLoader::refuse_circle(const JsonValue& json) {
-  std::string path = "'" + device_.name + "'";
-  const Mco305* at = &device_;
-  for (std::size_t i = 0; i <= kMaximumDevices && at != nullptr; ++i) {
-    const LeadingObject* const next =
-        at->master.follows != nullptr ? at->master.follows : at->master.encoder_output_of;
-    at = next != nullptr && next->kind == ObjectKind::MCO_305 ? static_cast<const Mco305*>(next) : nullptr;
-    if (at == nullptr) return;
-    path += " follows '" + at->name + "'";
-    if (at == &device_) return problems_.report(json, "devices follow each other in a circle: " + path);
-  }
 }
 
 template <std::size_t n>
@@ -382,11 +404,13 @@ void DeviceLoader::load(const JsonValue& json) {
   const Fields fields(json, keys::kObjects, variant_of(device_), problems_);
   if (const auto edition = read_value(fields, keys::kMco305["firmware"], loading_))
     device_.settings.later_edition = edition->integer != 0;
-  if (const JsonValue* const parameters = fields["parameters"]) load_parameters(*parameters, false);
+  if (const JsonValue* const parameters = fields["parameters"]) {
+    load_parameters(*parameters, false);
+    warn_of_windows(*parameters);
+  }
   if (const JsonValue* const drive = fields["drive"]) load_drive(*drive);
   if (const JsonValue* const master = fields["master"]) load_master(*master);
-  if (const JsonValue* const markers = fields["markers"])
-    read_struct(*markers, keys::kMarkers, device_.settings.markers, loading_);
+  if (const JsonValue* const markers = fields["markers"]) load_markers(*markers, device_.settings.markers);
   if (const JsonValue* const faults = fields["faults"])
     read_struct(*faults, keys::kDeviceFaults, device_.settings.faults, loading_);
   load_wiring(fields);

@@ -61,6 +61,7 @@ void load_sections(const JsonValue& root, const Loading& loading) {
   if (programs != nullptr) declare_instances(*programs, loading);
   if (objects != nullptr) load_objects(*objects, loading);
   load_transfer_areas({fields["transfer_areas"], fields["network"], objects}, loading);
+  if (objects != nullptr) refuse_circles(*objects, loading);
   if (const auto* const counts = fields["telegrams"])
     read_struct(*counts, keys::kSentTelegrams, loading.project.sent_tags, loading);
   if (const auto* const lines = fields["ascii"]) load_ascii_lines(*lines, loading);

@@ -107,6 +107,14 @@ const std::vector<Case>& cases() {
        "5: SET: parameter 32-99: error 112 when it runs; allowed: 32-00 to 33-91 as published, 1900 to 1999",
        112},
       {"SET VELRES 0", "12: SET: value 0: error 112 when it runs; allowed: 1 to 10000", 112},
+      {"SET SYNCFACTM 0",
+       "15: SET: value 0: error 112 when it runs; allowed: -1073741823 to 1073741823, not 0", 112},
+      {"SET SYNCFACTM 1073741824",
+       "15: SET: value 1073741824: SET takes it without a look at its range; allowed: -1073741823 to "
+       "1073741823, not 0"},
+      {"SET SYNCFACTS 1073741824",
+       "15: SET: value 1073741824: SET takes it without a look at its range; allowed: -1073741823 to "
+       "1073741823"},
       {"SET I_BREAK 13", "13: SET: value 13: error 112 when it runs; allowed: -12 to 12", 112},
       {"SET RAMPMIN 3600001",
        "13: SET: value 3600001: SET takes it without a look at its range; allowed: 1 to 3600000, in "

@@ -237,8 +237,12 @@ INSTANTIATE_TEST_SUITE_P(
     Keys, FollowingDevice,
     testing::Values(
         Refused{"/technology_objects/First/master/follows", "Second",
-                "devices follow each other in a circle: 'Second' follows 'First' follows 'Second'"},
-        Refused{"/technology_objects/Second/master/follows", "Second", "'Second' follows 'Second'"},
+                "/technology_objects/First/master/follows: devices follow each other in a circle: 'First' "
+                "follows 'Second', which follows 'First'; allowed: leave one of them out: 'follows' of "
+                "'First', 'follows' of 'Second'"},
+        Refused{"/technology_objects/Second/master/follows", "Second",
+                "/technology_objects/Second/master/follows: devices follow each other in a circle: 'Second' "
+                "follows 'Second'; allowed: leave it out: 'follows' of 'Second'"},
         Refused{"/technology_objects/Second/master/signal", "counts",
                 "allowed is one of 'follows', 'signal'"},
         Refused{"/technology_objects/Second/master/counts_per_unit",
@@ -249,6 +253,103 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"/technology_objects/Second/faults", {{"supply", "counts"}}, "a BOOL tag"},
         Refused{"/technology_objects/Stacker/leading_values/0/coupling", "delayed",
                 "allowed: 'setpoint', 'actual'"}));
+
+/// What is told of a project with objects beside a belt, one line each.
+std::string told_of(const Json& objects) {
+  Json json = project_of(objects);
+  json["technology_objects"]["Belt"] = belt();
+  std::string all;
+  for (const Problem& problem : load_project(json.dump()).problems)
+    all += problem.place + ": " + problem.text + "\n";
+  return all;
+}
+Json device_behind(const char* leading, const char* key = "follows") {
+  return device_with(kFollows, {{"master", {{key, leading}}}});
+}
+Json axis_behind(const Texts& leading) {
+  Json json = stacker("setpoint");
+  json["leading_values"] = Json::array();
+  for (const std::string& one : leading) json["leading_values"].push_back({{"to", one}});
+  return json;
+}
+
+TEST(DevicesInAProject, AreRefusedWhereAnAxisThatMayFollowThemLeadsThem) {
+  const std::string told =
+      "/technology_objects/Labeller/master/follows: a device leads itself through what it follows: "
+      "'Labeller' follows 'Stacker', which may follow 'Labeller'; allowed: leave one of them out: "
+      "'follows' of 'Labeller', 'Labeller' among the leading_values of 'Stacker'\n";
+  const Json device = device_behind("Stacker"), axis = axis_behind({"Belt", "Labeller"});
+  EXPECT_EQ(told_of({{"Labeller", device}, {"Stacker", axis}}), told);
+  EXPECT_EQ(told_of({{"Stacker", axis}, {"Labeller", device}}), told) << "whatever their order";
+}
+
+TEST(DevicesInAProject, AreRefusedInALongCircleOfDevicesAndAxesOnce) {
+  EXPECT_EQ(
+      told_of({{"Stacker", axis_behind({"Belt", "Packer"})},
+               {"Labeller", device_behind("Folder")},
+               {"Folder", axis_behind({"Stacker"})},
+               {"Filler", device_behind("Labeller")},
+               {"Packer", device_behind("Filler", "encoder_output_of")}}),
+      "/technology_objects/Labeller/master/follows: a device leads itself through what it follows: "
+      "'Labeller' follows 'Folder', which may follow 'Stacker', which may follow 'Packer', which follows "
+      "'Filler', which follows 'Labeller'; allowed: leave one of them out: 'follows' of 'Labeller', "
+      "'Stacker' among the leading_values of 'Folder', 'Packer' among the leading_values of "
+      "'Stacker', 'encoder_output_of' of 'Packer', 'follows' of 'Filler'\n");
+}
+
+TEST(DevicesInAProject, AreRefusedInEachOfTwoCircles) {
+  const std::string told = told_of({{"First", device_behind("Stacker")},
+                                    {"Second", device_behind("Folder")},
+                                    {"Stacker", axis_behind({"First"})},
+                                    {"Folder", axis_behind({"Stacker", "Second"})}});
+  EXPECT_NE(told.find("'First' follows 'Stacker', which may follow 'First'"), std::string::npos) << told;
+  EXPECT_NE(told.find("'Second' follows 'Folder', which may follow 'Second'"), std::string::npos) << told;
+}
+
+TEST(DevicesInAProject, AreRefusedInACircleOverAnEncoderAtAnAxis) {
+  const Json wheel = {{"type", "TO_ExternalEncoder"},
+                      {"encoder", {{"model", "simulated"}, {"follows", "Stacker"}}}};
+  EXPECT_EQ(
+      told_of(
+          {{"Labeller", device_behind("Wheel")}, {"Wheel", wheel}, {"Stacker", axis_behind({"Labeller"})}}),
+      "/technology_objects/Labeller/master/follows: a device leads itself through what it follows: "
+      "'Labeller' follows 'Wheel', which sits on 'Stacker', which may follow 'Labeller'; allowed: leave "
+      "one of them out: 'follows' of 'Labeller', 'follows' of 'Wheel', 'Labeller' among the "
+      "leading_values of 'Stacker'\n");
+}
+
+TEST(DevicesInAProject, AreRefusedInACircleOverALeadingAxisProxy) {
+  Json json = project_of({{"Line", {{"type", "TO_LeadingAxisProxy"}}},
+                          {"Labeller", device_behind("Line")},
+                          {"Stacker", axis_behind({"Labeller"})}});
+  json["technology_objects"]["Stacker"]["config"]["CrossPlcSynchronousOperation"] = {
+      {"Interface[1]", {{"EnableLeadingValueOutput", true}}}};
+  json["transfer_areas"] = {{"line", {{"from", "Stacker"}, {"to", "Line"}}}};
+  const LoadedProject loaded = load_project(json.dump());
+  ASSERT_EQ(loaded.problems.size(), 1u);
+  EXPECT_EQ(loaded.problems[0].text,
+            "a device leads itself through what it follows: 'Labeller' follows 'Line', which has the value "
+            "of 'Stacker', which may follow 'Labeller'; allowed: leave one of them out: 'follows' of "
+            "'Labeller', the transfer area 'line', 'Labeller' among the leading_values of 'Stacker'");
+}
+
+// Whether axes follow each other is decided by the jobs of a run (16#8019).
+TEST(DevicesInAProject, MayFollowAxesThatMayFollowEachOther) {
+  EXPECT_EQ(told_of({{"Stacker", axis_behind({"Folder"})},
+                     {"Folder", axis_behind({"Belt", "Stacker", "Packer"})},
+                     {"Labeller", device_behind("Stacker")},
+                     {"Packer", device_behind("Belt")}}),
+            "");
+}
+
+TEST(DevicesInAProject, MayStandBetweenAxes) {
+  EXPECT_EQ(told_of({{"Labeller", device_behind("Belt")},
+                     {"Filler", device_behind("Labeller")},
+                     {"Stacker", axis_behind({"Belt", "Labeller", "Filler"})},
+                     {"Folder", axis_behind({"Stacker", "Labeller"})},
+                     {"Packer", device_behind("Folder")}}),
+            "");
+}
 
 }  // namespace
 }  // namespace lockstep::device_following_test

@@ -167,6 +167,38 @@ TEST(DeviceInAProject, TellsHowManyLinesAreLost) {
   EXPECT_EQ(events.lost(), 0u);
 }
 
+/// What is warned of a device with more in its place, one line each.
+std::string warned_of(const Json& device) {
+  Json json = project_with(kMoves);
+  json["technology_objects"]["Lift"].merge_patch(device);
+  std::string all;
+  for (const Problem& problem : load_project(json.dump()).warnings)
+    all += problem.place + ": " + problem.text + "\n";
+  return all;
+}
+
+// Published: 0 to the distance of the markers (33-21, 33-22).
+TEST(DeviceInAProject, IsWarnedOfWindowsThatAreWiderThanTheDistanceOfTheirMarkers) {
+  const std::string at = "/technology_objects/Lift/parameters/";
+  EXPECT_EQ(warned_of({{"parameters", {{"SYNCMWINM", 4096}, {"SYNCMWINS", 4096}}}}), "");
+  EXPECT_EQ(warned_of({{"parameters", {{"SYNCMWINM", 4097}}}}),
+            at + "SYNCMWINM: 33-21 SYNCMWINM = 4097 is wider than the distance of the markers; allowed: 0 to "
+                 "4096, which is 33-17 SYNCMPULSM\n");
+  EXPECT_EQ(warned_of({{"parameters", {{"33-22", 500}, {"SYNCMPULSS", 400}, {"SYNCMPULSM", 400}}}}),
+            at + "33-22: 33-22 SYNCMWINS = 500 is wider than the distance of the markers; allowed: 0 to 400, "
+                 "which is 33-18 SYNCMPULSS\n");
+}
+
+TEST(DeviceInAProject, IsWarnedOfMarkersThatLieOffByMoreThanHalfTheirPeriod) {
+  const std::string told =
+      " is more than half the period: markers may change places; allowed without this warning: 0 to 2000\n";
+  EXPECT_EQ(warned_of({{"markers", {{"period", 4000}, {"noise", 2000}}}}), "");
+  EXPECT_EQ(warned_of({{"markers", {{"period", 4000}, {"noise", 3000}}}}),
+            "/technology_objects/Lift/markers/noise: 3000" + told);
+  EXPECT_EQ(warned_of({{"master", {{"markers", {{"period", 4000}, {"noise", 1e12}}}}}}),
+            "/technology_objects/Lift/master/markers/noise: 1000000000000.0" + told);
+}
+
 struct Refused {
   const char* place;
   Json value;
