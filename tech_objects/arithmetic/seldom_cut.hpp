@@ -12,7 +12,7 @@ namespace detail {
 }
 }  // namespace detail
 
-/// The same as `std::clamp(value, -bound, bound)`, to the bit. What is computed with the result does not wait
+/// `std::clamp(value, -bound, bound)`, to the bit. What is computed with the result does not wait
 /// for the bounds, as it has to for a minimum and a maximum: the processor goes on with the value, and begins
 /// again where it is beyond them. Where that is so in every other step `std::clamp` is quicker.
 /// @param bound ≥ 0

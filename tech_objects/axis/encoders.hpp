@@ -61,7 +61,7 @@ class Encoders {
   AxisPosition position_at(const DoubleDouble& distance) const noexcept {
     return advanced(origin_, distance, modulo_);
   }
-  /// The same in each servo cycle: it is brought onto the ring only where it leaves the turn of the last one.
+  /// `position_at` of a servo cycle: brought onto the ring only where it leaves the turn of the last cycle.
   AxisPosition read_position(const DoubleDouble& distance) noexcept {
     const double value = rounded_sum(distance, on_turn_);
     return modulo_.contains(value) ? AxisPosition{turn_, value} : read_on_another_turn(distance);
@@ -117,8 +117,7 @@ class Encoders {
     double lent = 0.0;      // by what MC_SetSensor has shifted an absolute one, until it is left [u]
     double ratio = 1.0;     // [u] that it tells over one unit of the machine
     double start = 0.0;     // what it tells where the machine is at the beginning, as it lies [u]
-    bool exists = false;
-    bool absolute = false;
+    bool exists = false, absolute = false;
     bool fails = false;   // in this cycle
     bool failed = false;  // as the data block shows it
   };
@@ -140,10 +139,9 @@ class Encoders {
   double sign_ = 1.0;     // of the operative one
   std::size_t operative_ = 0;
   Modulo modulo_;
-  std::int64_t turn_ = 0;  // on which the axis has been read last …
-  DoubleDouble on_turn_;   // … and `origin_`, seen from there [u]
-  bool several_ = false;
-  bool lost_ = false;
+  std::int64_t turn_ = 0;  // on which the axis has been read last
+  DoubleDouble on_turn_;   // `origin_`, seen from `turn_` [u]
+  bool several_ = false, lost_ = false;
 
   double cycle_ = 0.001;  // of the servo [s]
   std::array<Encoder, kCount> encoders_;

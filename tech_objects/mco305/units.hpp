@@ -30,7 +30,7 @@ inline std::int64_t counts_of(double position) noexcept {
 inline std::int64_t nearest_count(double position) noexcept {
   return counts_of(position + 0.5);
 }
-/// `nearest_count` as a double: quicker where the position is not half way between two counts.
+/// `nearest_count` as a double: quicker where the position is not in the middle between two counts.
 inline double nearest_whole(double position) noexcept {
   constexpr double kFar = 2251799813685248.0, kEdge = 0.49;  // kFar: 2⁵¹
   const double whole = nearest(position);

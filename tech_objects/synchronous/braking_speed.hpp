@@ -9,8 +9,10 @@
 namespace lockstep {
 
 namespace detail {
-/// Out of the way: seldom needed, and where the processor has no instruction for it a call.
-[[gnu::noinline, gnu::cold]] inline double floor(double value) noexcept { return std::floor(value); }
+/// Apart from the other code: seldom needed, and where the processor has no instruction for it a call.
+[[gnu::noinline, gnu::cold]] inline double floor(double value) noexcept {
+  return std::floor(value);
+}
 }  // namespace detail
 
 /// So fast that whole steps of braking behind this one end at the distance; velocities are distances per

@@ -43,9 +43,9 @@ class PlainPursuit {
   /// A velocity within limits. @param rest 0: the target is met, and goes along  @param target_velocity of it
   static double bounded(double wanted, double rest, double target_velocity,
                         const PursuitLimits& limits) noexcept {
-    const bool both_ways_alike = limits.band < 0.0 && limits.reversal == PursuitLimits::Reversal::free;
-    return both_ways_alike ? seldom_cut(wanted, limits.velocity)
-                           : bounded_by_all(wanted, rest, target_velocity, limits);
+    const bool symmetric = limits.band < 0.0 && limits.reversal == PursuitLimits::Reversal::free;
+    return symmetric ? seldom_cut(wanted, limits.velocity)
+                     : bounded_by_all(wanted, rest, target_velocity, limits);
   }
 
  private:

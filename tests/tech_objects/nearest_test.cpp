@@ -1,4 +1,6 @@
 // What is computed by a shorter way than its definition, against the definition.
+#include "tech_objects/arithmetic/nearest.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <random>
 #include <vector>
 
-#include "tech_objects/arithmetic/nearest.hpp"
 #include "tech_objects/arithmetic/seldom_cut.hpp"
 #include "tech_objects/mco305/units.hpp"
 #include "tech_objects/synchronous/braking_speed.hpp"
@@ -17,7 +18,9 @@
 namespace lockstep {
 namespace {
 
-std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+std::uint64_t bits(double value) {
+  return std::bit_cast<std::uint64_t>(value);
+}
 
 // Whole numbers, halves and quarters of all sizes, and what lies beside them.
 std::vector<double> near_edges() {
