@@ -95,6 +95,7 @@ TEST_F(DeviceOverModbus, GivesProcessDataToItsProgramAndHasItsAnswer) {
 TEST_F(DeviceOverModbus, HasParametersByTheirNumbers) {
   EXPECT_EQ(bus.parameter(3317), 4000);
   EXPECT_EQ(bus.parameter(1900), 20);
+  ASSERT_TRUE(wait_until([&] { return bus.came(102) == 20; })) << "its program listens";
   EXPECT_EQ(bus.set_parameter(1900, 1234), 0);
   EXPECT_EQ(bus.set_parameter(3317, 4321), 0);
   EXPECT_TRUE(wait_until([&] { return bus.came(102) == 1234 && bus.came(101) == 4321; }));
