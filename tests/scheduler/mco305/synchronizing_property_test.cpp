@@ -159,6 +159,48 @@ TEST(Mco305SynchronizingProperties, TheSetPositionIsContinuousInEveryChangeOfMod
   });
 }
 
+// With a drive it is the machine that must not be thrown: in SYNCV the set position is where the axis is.
+void throw_no_machine(std::uint64_t seed) {
+  Random random(seed);
+  mco305::DeviceSettings settings;
+  settings.has_drive = true;
+  settings.drive.time_constant = 0.003;
+  settings.markers = {.period = between(random, 300, 1500) * 1.0, .noise = below(random, 40) * 1.0};
+  settings.master_marks = settings.markers;
+  Device device;
+  prepare(device, settings);
+  for (const auto& [number, value] : {std::pair{mco305::kFFVel, 10'486},
+                                      {mco305::kMarkerTypeMaster, 2},
+                                      {mco305::kMarkerTypeSlave, 2},
+                                      {mco305::kSyncMPulsM, static_cast<int>(settings.markers.period)},
+                                      {mco305::kSyncMPulsS, static_cast<int>(settings.markers.period)}})
+    ASSERT_EQ(device.set_parameter(number, value), 0);
+  const int acceleration = between(random, 5, 100);
+  device.set_acceleration(acceleration);
+  device.set_deceleration(acceleration);
+  const double change = acceleration * 0.2 / 100.0;
+  // Single counts of the target, and what the following error has asked of the controller.
+  const double steepest = change + 2.0 * (change + 1.0) + 1.0;
+  Master master(random);
+  double place = device.machine_position(), velocity = 0.0;
+  for (int i = 0; i < 600; ++i) {
+    if (below(random, 60) == 0) change_mode(device, random);
+    if (below(random, 60) == 0) set_any(device, random);
+    master.step(device);
+    device.servo(true);
+    const double now = device.machine_position() - place;
+    ASSERT_LE(std::abs(now - velocity), steepest) << "in step " << i;
+    velocity = now;
+    place += now;
+  }
+}
+
+TEST(Mco305SynchronizingProperties, AMachineIsThrownByNoChangeOfMode) {
+  constexpr int kTenth = 10;
+  test::for_each_seed(1, test::cases(kUsualCases / kTenth, kSoakCases / kTenth),
+                      [](const test::Case& one) { throw_no_machine(one.seed); });
+}
+
 // With a master of whole counts in a step nothing but band and reversal bounds the way into an offset.
 void keep_band_and_reversal(std::uint64_t seed) {
   Random random(seed);
