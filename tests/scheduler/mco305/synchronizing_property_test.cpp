@@ -190,6 +190,9 @@ void throw_no_machine(std::uint64_t seed) {
     device.servo(true);
     const double now = device.machine_position() - place;
     ASSERT_LE(std::abs(now - velocity), steepest) << "in step " << i;
+    // At 100 qc/ms a drive of 3 ms is 300 qc behind.
+    ASSERT_LE(std::abs(device.set_position() - static_cast<double>(device.actual_position())), 500.0)
+        << "in step " << i;
     velocity = now;
     place += now;
   }
