@@ -97,7 +97,8 @@ class Synchronization {
   /// SYNCMARKERSTART, while SYNCM follows: the next markers are the first ones, wherever they lie. The set
   /// position does not step. @param whole the start behaviour, the filter and the flags begin anew as well
   void restart_markers(bool whole) noexcept;
-  const MarkerFilter& filter() const noexcept { return filter_; }
+  /// What it goes by, or what SYNCMFPAR 64 averages meanwhile.
+  const MarkerFilter& filter() const noexcept { return averages_ && !by_markers() ? averaged_ : filter_; }
   double slave_spacing() const noexcept { return slave_window_.spacing(); }    ///< [qc]
   double master_spacing() const noexcept { return master_window_.spacing(); }  ///< [qc]
   double master_velocity() const noexcept { return velocity_; }                ///< smoothed [qc/ms]
@@ -110,6 +111,7 @@ class Synchronization {
 
   static constexpr std::int32_t kClearable = kMasterHit | kSlaveHit | kMasterMissed | kSlaveMissed;
 
+  bool by_markers() const noexcept { return following_ && mode_ == SyncMode::kMarkers; }
   double filter_time(double resolution) const noexcept;
   double wanted_offset() const noexcept;
   double pair_offset() const noexcept;

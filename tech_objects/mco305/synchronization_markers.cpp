@@ -73,9 +73,14 @@ MarkerFilterSettings Synchronization::filter_settings() const noexcept {
           .looks_at_distance = (filter_bits_ & kOnlySmoothing) == 0};
 }
 
+/// What is missing is told by the marker behind it, while SYNCM does not tell it itself.
 void Synchronization::average_markers(const MasterInput& master) noexcept {
   if (!(averaged_.distance() > 0.0)) averaged_.begin(master_tolerance_.distance);
-  averaged_window_.missed(static_cast<double>(master.position()), master_tolerance_);
+  constexpr int kInARow = 64;
+  int missed = 0;
+  while (averaged_window_.missed(static_cast<double>(master.position()), master_tolerance_))
+    if (++missed == kInARow) averaged_window_.begin();
+  if (!by_markers()) hits_ = missed > 0 ? hits_ | kMasterMissed : hits_ & ~kMasterMissed;
   for (std::size_t i = 0; i < master.mark_count(); ++i) {
     if (averaged_window_.take(master.mark(i), master_tolerance_) == MarkerWindow::Verdict::ignored) continue;
     averaged_.take_spacing(std::abs(averaged_window_.spacing()), static_cast<double>(master.moved()),

@@ -572,10 +572,44 @@ TEST(Mco305Following, AveragesMarkersWhileItDoesNotFollow) {
       for (int i = 0; i < steps; ++i) turned += 20, run.step();
     };
     turn(100'000);  // some 495 markers
+    EXPECT_NEAR(run.system_variable(4238), bits == 0 ? 0 : 4040, 3) << "what is averaged is told";
     run.device().io().set_input(1, true);
     turn(1000);
     EXPECT_NEAR(run.system_variable(4238), bits == 0 ? 4000 : 4040, 3);
     EXPECT_NEAR(run.system_variable(4244), bits == 0 ? 0 : -649, 30);
+  }
+}
+
+// EN 33-28: "Marker averaging and marker check are also executed when SYNCM is inactive."
+TEST(Mco305Following, ChecksMarkersWhileItDoesNotFollow) {
+  constexpr std::int32_t kMissed = 32;
+  for (const int bits : {0, 64}) {
+    Following run;
+    DINT turned = 0;
+    bool missing = false;
+    run.object.master.signal = &turned;
+    run.object.settings.master_marks = {.period = 4000.0, .missing = &missing};
+    for (const auto& [name, value] : {std::pair{"SYNCMTYPM", 2.0},
+                                      {"SYNCMPULSM", 4000.0},
+                                      {"SYNCMWINM", 200.0},
+                                      {"SYNCMFTIME", 1000.0},
+                                      {"SYNCMFPAR", bits * 1.0}})
+      run.set(name, value);
+    run.begin_with("");
+    const auto turn = [&](int markers) {
+      for (int i = 0; i < markers * 200; ++i) turned += 20, run.step();
+    };
+    for (const int gap : {1, 3, 100}) {
+      turn(10);
+      EXPECT_EQ(run.device().sync_status() & kMissed, 0) << gap;
+      missing = true;
+      turn(gap);
+      missing = false;
+      turn(1);
+      EXPECT_EQ(run.device().sync_status() & kMissed, bits == 0 ? 0 : kMissed) << gap;
+      turn(1);
+      EXPECT_EQ(run.device().sync_status() & kMissed, 0) << gap;
+    }
   }
 }
 
