@@ -5,8 +5,7 @@
 
 #include "tests/scheduler/mco305/device_run.hpp"
 
-namespace lockstep {
-namespace following_test {
+namespace lockstep::following_test {
 namespace {
 
 /// A device with a virtual master of 500 lines a turn, and the usual 100 qc/ms.
@@ -728,5 +727,4 @@ TEST(Mco305Following, CalmsDownWhatMarkersDoToItsVelocity) {
 }
 
 }  // namespace
-}  // namespace following_test
-}  // namespace lockstep
+}  // namespace lockstep::following_test
