@@ -366,6 +366,12 @@ TEST(MarkerTrack, HasWhatMachinesSufferFrom) {
             (std::vector<double>{1800.0, 4000.0, 5800.0}));
   EXPECT_EQ(passed({.period = 4000.0, .twice = &yes}, 7999.0, 1.0),
             (std::vector<double>{400.0, 4000.0, 4400.0}));
+  std::vector<double> backwards;
+  mco305::MarkerTrack track;
+  track.configure({.period = 4000.0, .twice = &yes});
+  for (double at = 0.0; at > -7999.0; at -= 1.0)
+    track.pass(at, at - 1.0, [&](double place) { backwards.push_back(place); });
+  EXPECT_EQ(backwards, (std::vector<double>{-400.0, -4000.0, -4400.0})) << "behind it, whichever way it goes";
   // One count in a hundred does not get through.
   const auto slipped = passed({.period = 3960.0, .slip = 0.01}, 12'500.0, 10.0);
   ASSERT_EQ(slipped.size(), 3u);
